@@ -17,7 +17,7 @@
 //! | `mir`, `cuts` | cuts at the root by mixed-integer rounding |
 //! | `inverse`, `shared`, `working_set` | the matrices of a strictly convex quadratic program |
 //! | `dual_active_set`, `activation`, `refine` | its solution |
-//! | `relaxation`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |
+//! | `relaxation`, `proximal`, `interior` | the relaxation of a node, also where Q is singular, and where many rows are active |
 //! | `safe_bound` | lower bounds that rounding errors cannot make false |
 //! | `pseudo_costs`, `branching`, `node`, `tree` | the search |
 //! | `rounds` | several nodes at the same time |
@@ -49,6 +49,7 @@ mod perspective;
 mod presolve;
 mod primal;
 mod propagate;
+mod proximal;
 mod pseudo_costs;
 mod record;
 mod recorded;

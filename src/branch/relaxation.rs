@@ -1,17 +1,15 @@
 //! The continuous relaxation of a node, and its bound.
 //!
 //! The dual active-set method needs a Hessian that is definite. Where it is not, a small multiple of a diagonal
-//! is added and taken out again by proximal steps (`rockafellar1976`): each step minimises
-//! `E(x) + 1/2 (x - y)' D (x - y)`, with `y` the point of the step before. On a linear part one or two steps
-//! are exact.
+//! is added and taken out again by [proximal steps](super::proximal). On a linear part one or two of them are exact.
 
 use super::dual_active_set::{Active, DualActiveSet, Outcome};
 use super::form::{Form, Interval};
 use super::interior::{self, Ended};
 use super::propagate::Propagator;
+use super::proximal::{Led, Proximal};
 use super::safe_bound::safe_bound;
 use super::shared::Shared;
-use super::working_set::Ldl;
 use crate::proof::{Multiplied, Step};
 
 /// The diagonal added to a singular block, relative to the size of the objective. A smaller one takes fewer proximal
@@ -159,7 +157,7 @@ impl<'a> Relaxation<'a> {
         if let Some(solved) = self.solve_inside(cutoff, boxes) {
             return solved;
         }
-        let Some(mut centre) = self.centre.take() else {
+        let Some(centre) = self.centre.take() else {
             let level = cutoff - form.constant;
             return match self.solver.solve(level + 1e-9 * level.abs(), self.most) {
                 Outcome::Optimal => Relaxed::Solved {
@@ -176,15 +174,9 @@ impl<'a> Relaxation<'a> {
         };
         let mut best = f64::NEG_INFINITY;
         let mut result = None;
-        let mut mixing = Mixing::default();
-        let mut last = Vec::new();
+        let mut steps = Proximal::from(centre);
         for _ in 0..STEPS {
-            let gradient = form
-                .gradient
-                .iter()
-                .zip(&self.solver.inverse().added)
-                .zip(&centre);
-            let gradient = gradient.map(|((q, added), y)| q - added * y).collect();
+            let gradient = steps.gradient(form, &self.solver.inverse().added);
             self.solver.set_gradient(gradient);
             let before = self.solver.iterations;
             match self.solver.solve(f64::INFINITY, self.most) {
@@ -203,49 +195,34 @@ impl<'a> Relaxation<'a> {
                 result = Some(Relaxed::Cutoff { bound: best });
                 break;
             }
-            let energy = form.energy(self.solver.point());
-            let moved = self.solver.point().iter().zip(&centre);
-            let moved = moved.map(|(x, y)| (x - y).abs() / x.abs().max(1.0));
-            let moved = moved.fold(0.0, f64::max);
-            let step = self.solver.point().iter().zip(&centre).map(|(x, y)| x - y);
-            let step: Vec<f64> = step.collect();
-            let is_repeated = moved > MOVED && is_same(&step, &last);
-            if let Some(ray) = ray(form, self.solver.limits(), step.clone(), is_repeated) {
-                result = Some(Relaxed::Unbounded(ray));
-                break;
-            }
-            if self.solver.iterations > before + 1 {
-                mixing = Mixing::default();
-            }
-            let more = match is_repeated {
-                true => steps_within(form, self.solver.limits(), self.solver.point(), &step),
-                false => 0.0,
-            };
-            if more > 0.0 && more.is_finite() {
-                for ((y, x), d) in centre.iter_mut().zip(self.solver.point()).zip(&step) {
-                    *y = x + BEYOND * more * d;
+            let (point, limits) = (self.solver.point(), self.solver.limits());
+            let is_new = self.solver.iterations > before + 1;
+            let added = &self.solver.inverse().added;
+            let has_moved = match steps.follow(form, limits, added, point, is_new) {
+                Led::To { has_moved } => has_moved,
+                Led::Away(ray) => {
+                    result = Some(Relaxed::Unbounded(ray));
+                    break;
                 }
-                mixing = Mixing::default();
-            } else {
-                mixing.next(
-                    &mut centre,
-                    self.solver.point(),
-                    &self.solver.inverse().added,
-                );
-            }
-            last = step;
-            let mut close = CLOSE * energy.abs().max(1e-3);
-            if cutoff.is_finite() && !self.is_integral() {
-                // The node is branched on whatever further steps find.
-                let missing = (PART * (cutoff - energy)).min(ROUGH * energy.abs());
-                close = close.max(missing);
-            }
-            if energy - best <= close || moved <= MOVED {
+            };
+            if !has_moved || self.is_close(best, cutoff) {
                 break;
             }
         }
-        self.centre = Some(centre);
+        self.centre = Some(steps.centre);
         result.unwrap_or(Relaxed::Solved { bound: best })
+    }
+
+    /// Whether the bound is as close to the energy of the solver's point as further steps would matter.
+    fn is_close(&self, bound: f64, cutoff: f64) -> bool {
+        let energy = self.solver.form().energy(self.solver.point());
+        let mut close = CLOSE * energy.abs().max(1e-3);
+        if cutoff.is_finite() && !self.is_integral() {
+            // The node is branched on whatever further steps find.
+            let missing = (PART * (cutoff - energy)).min(ROUGH * energy.abs());
+            close = close.max(missing);
+        }
+        energy - bound <= close
     }
 
     /// Whether further steps may leave all integers of the solver's point integral.
@@ -317,165 +294,6 @@ impl<'a> Relaxation<'a> {
     pub fn active(&self) -> &[Active] {
         self.solver.active()
     }
-}
-
-/// The steps that mixing remembers.
-const REMEMBERED: usize = 6;
-
-/// A step whose square has changed by less than this part is the same as before: so are the steps along a ray.
-const CHANGED: f64 = 1e-12;
-
-/// The next centre from the last ones, so that proximal steps converge like a Krylov method once the active rows
-/// stay the same (Anderson mixing, `walker2011`).
-#[derive(Debug, Default)]
-struct Mixing {
-    /// Points and steps, in a cycle.
-    points: Vec<Vec<f64>>,
-    steps: Vec<Vec<f64>>,
-    next: usize,
-}
-
-impl Mixing {
-    /// Replaces the centre by the next one. `point` is what the proximal step has found, `weights` give its norm.
-    fn next(&mut self, centre: &mut [f64], point: &[f64], weights: &[f64]) {
-        let step: Vec<f64> = point.iter().zip(&*centre).map(|(x, y)| x - y).collect();
-        let product = |a: &[f64], b: &[f64]| -> f64 {
-            let terms = a.iter().zip(b).zip(weights);
-            terms.map(|((a, b), w)| a * b * w).sum()
-        };
-        let len = product(&step, &step);
-        centre.copy_from_slice(point);
-        let k = self.steps.len();
-        let difference = |others: &[Vec<f64>], own: &[f64]| -> Vec<Vec<f64>> {
-            let minus = |other: &Vec<f64>| own.iter().zip(other).map(|(a, b)| a - b).collect();
-            others.iter().map(minus).collect()
-        };
-        let changes = difference(&self.steps, &step);
-        let mut factor = Ldl::default();
-        let mut used = Vec::new();
-        for (i, change) in changes.iter().enumerate() {
-            let products: Vec<f64> = used
-                .iter()
-                .map(|&j: &usize| product(change, &changes[j]))
-                .collect();
-            let square = product(change, change);
-            let (row, left) = factor.next_row(&products, square);
-            if left > 1e-10 * square && square > CHANGED * len {
-                factor.append(row, left);
-                used.push(i);
-            }
-        }
-        let mut weights: Vec<f64> = used.iter().map(|&i| product(&changes[i], &step)).collect();
-        factor.solve(&mut weights);
-        for (&i, weight) in used.iter().zip(&weights) {
-            for (y, (x, old)) in centre.iter_mut().zip(point.iter().zip(&self.points[i])) {
-                *y -= weight * (x - old);
-            }
-        }
-        if k < REMEMBERED {
-            self.points.push(point.to_vec());
-            self.steps.push(step);
-        } else {
-            self.points[self.next].copy_from_slice(point);
-            self.steps[self.next] = step;
-            self.next = (self.next + 1) % REMEMBERED;
-        }
-    }
-}
-
-/// A step below this part of all values is none.
-const MOVED: f64 = 1e-10;
-
-/// Repeated steps go beyond the limit by this factor, so that it does not lie within the tolerance of its row.
-const BEYOND: f64 = 1.001;
-
-/// Steps that differ by less than this part are the same: mixing makes no use of their difference.
-const SAME: f64 = 1e-6;
-
-/// A component of a direction below this part of the largest is zero.
-const STILL: f64 = 1e-7;
-
-/// Whether a step is the same as the last one. Along a curved direction, steps become shorter.
-fn is_same(step: &[f64], last: &[f64]) -> bool {
-    let differences = step.iter().zip(last).map(|(a, b)| (a - b).abs());
-    let largest = step.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-    !last.is_empty() && differences.fold(0.0, f64::max) <= SAME * largest
-}
-
-/// How many more steps stay within the limits. Where steps are all the same, nothing else ends them.
-fn steps_within(form: &Form, limits: &[Interval], point: &[f64], step: &[f64]) -> f64 {
-    let within = |value: f64, rate: f64, size: f64, sides: Interval| {
-        let side = if rate > 0.0 { sides.upper } else { sides.lower };
-        match rate.abs() <= STILL * size {
-            true => f64::INFINITY,
-            false => ((side - value) / rate).max(0.0),
-        }
-    };
-    let largest = step.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-    let unknowns = point.iter().zip(step).zip(limits);
-    let unknowns = unknowns.map(|((&x, &d), &sides)| within(x, d, largest, sides));
-    let rows = (0..).zip(&form.row_limits).map(|(i, &sides)| {
-        let (mut value, mut rate, mut size) = (0.0, 0.0, 0.0);
-        for (j, a) in form.rows.row(i) {
-            value += a * point[j];
-            rate += a * step[j];
-            size += (a * step[j]).abs();
-        }
-        within(value, rate, size, sides)
-    });
-    unknowns.chain(rows).fold(f64::INFINITY, f64::min)
-}
-
-/// The direction, scaled to the largest absolute value 1, if the energy falls along it for ever: it has no
-/// curvature, a negative slope, and leaves no limits. Its length must be larger than all widths of limits, or be that of
-/// the step before.
-fn ray(
-    form: &Form,
-    limits: &[Interval],
-    mut direction: Vec<f64>,
-    is_repeated: bool,
-) -> Option<Vec<f64>> {
-    let largest = direction.iter().fold(0.0, |m: f64, d| m.max(d.abs()));
-    let size = form.limits.iter().map(|l| match l.width() {
-        width if width.is_finite() => width,
-        _ => 0.0,
-    });
-    if largest <= size.fold(1.0, f64::max) && !is_repeated {
-        return None;
-    }
-    direction.iter_mut().for_each(|d| {
-        *d /= largest;
-        if d.abs() <= STILL {
-            *d = 0.0;
-        }
-    });
-    let leaves = |d: f64, size: f64, limits: Interval| {
-        (d > STILL * size && limits.upper.is_finite())
-            || (d < -STILL * size && limits.lower.is_finite())
-    };
-    if direction
-        .iter()
-        .zip(limits)
-        .any(|(&d, &l)| leaves(d, 1.0, l))
-    {
-        return None;
-    }
-    for (i, &sides) in form.row_limits.iter().enumerate() {
-        let terms = form.rows.row(i).map(|(j, a)| a * direction[j]);
-        let (sum, size) = terms.fold((0.0, 0.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
-        if leaves(sum, size, sides) {
-            return None;
-        }
-    }
-    let terms = form.gradient.iter().zip(&direction).map(|(q, d)| q * d);
-    let (slope, size) = terms.fold((0.0, 0.0), |(s, m): (f64, f64), t| (s + t, m + t.abs()));
-    let curved = form.hessian.mul_symmetric(&direction);
-    let most = form
-        .hessian
-        .entries()
-        .fold(0.0, |m: f64, (_, _, v)| m.max(v.abs()));
-    let is_flat = curved.iter().all(|c| c.abs() <= STILL * most);
-    (slope < -STILL * size && is_flat).then_some(direction)
 }
 
 #[cfg(test)]
