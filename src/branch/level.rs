@@ -3,8 +3,7 @@
 use super::form::{Form, Interval};
 use super::relaxation::{Relaxation, regularization};
 use super::shared::Shared;
-use crate::error::Conflicting;
-use crate::error::Result;
+use crate::error::{Conflicting, Result};
 use crate::linalg::{Cholesky, Sparse};
 
 /// Unknowns and how far they move. None is zero.

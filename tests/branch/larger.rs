@@ -3,7 +3,8 @@
 use super::instance::{Instance, NONE, Row};
 use super::random::Random;
 use super::{
-    Draft, bounds, chance, equalities, linear, ranges, singular, some, switches, unknowns, whole,
+    Draft, bounds, chance, equalities, free, linear, ranges, singular, some, switches, unknowns,
+    whole,
 };
 
 /// Five to nine binaries in sets, covers, choices, knapsacks and implications, and up to two reals.
@@ -63,6 +64,44 @@ fn binary_row(random: &mut Random, draft: &mut Draft, count: usize) {
             }
         }
     }
+}
+
+/// Demands of some times, from what is stored and from what is made where a binary allows it. The unknowns of a time
+/// are what is made, what is stored after it, and the binary.
+pub fn lots(seed: u64) -> Instance {
+    let random = &mut Random::new(seed);
+    let times = 2 + random.below(2);
+    let n = 3 * times;
+    let most = 6.0 + random.below(4) as f64;
+    let mut of = free(random, (0..n).map(|j| j % 3 == 2).collect());
+    of.lower.fill(0.0);
+    for is_made in (2..n).step_by(3) {
+        of.upper[is_made] = 1.0;
+    }
+    for time in 0..times {
+        let (made, stored, is_made) = (3 * time, 3 * time + 1, 3 * time + 2);
+        of.linear[made] = random.below(5) as f64 / 4.0;
+        of.linear[is_made] = 2.0 + random.below(8) as f64;
+        of.hessian[made][made] = 0.25;
+        of.hessian[stored][stored] = [0.5, 1.0][random.below(2)];
+        let (mut balance, mut limit) = (vec![0.0; n], vec![0.0; n]);
+        (balance[made], balance[stored]) = (1.0, -1.0);
+        if time > 0 {
+            balance[stored - 3] = 1.0;
+        }
+        (limit[made], limit[is_made]) = (1.0, -most);
+        let demand = random.below(4) as f64;
+        let rows = [(balance, demand, demand, true), (limit, -NONE, 0.0, false)];
+        of.rows
+            .extend(rows.map(|(coefficients, lower, upper, is_constraint)| Row {
+                coefficients,
+                lower,
+                upper,
+                is_constraint,
+            }));
+    }
+    of.rows.sort_by_key(|row| !row.is_constraint);
+    of
 }
 
 /// Two problems side by side, which a row or a square may link.
